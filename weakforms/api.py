@@ -26,9 +26,7 @@ def require_environment() -> Any:
 
         # This comes first: a .petscrc in the current folder, written by anybody, could load a library.
         petsc4py.init(["weakforms", "-skip_petscrc"], comm=world())
-        from weakforms.problems import registry
-
-        registry.problems()
+        from weakforms.problems import branch_problem, registry  # noqa: F401
     except ImportError as error:
         missing = (error.name or str(error)).partition(".")[0]
         raise EnvironmentLackError(

@@ -170,7 +170,7 @@ def test_a_description_without_a_problem_is_an_error(tree):
         right.replace("    about, parameters, numerics =", "    described, parameters, numerics =")
     )
     try:
-        said = run(tree, "show", "tube", status=1)
+        said = run(tree, "show", "half_balloon", status=1)
     finally:
         path.write_text(right, "utf-8")
     assert "no class has about = About('half_balloon', ...)" in said

@@ -18,29 +18,39 @@ if TYPE_CHECKING:
 @cache
 def abouts() -> dict[str, About]:
     """What is said of every problem, by name: the values of type ``About`` of all modules ``about``."""
-    modules = [import_module(name) for name in _modules() if name.endswith(".about")]
-    found = [value for module in modules for value in vars(module).values() if isinstance(value, About)]
-    return {about.name: about for about in found}
+    return {name: about for name, (about, _) in _placed().items()}
 
 
 @cache
+def _placed() -> dict[str, tuple[About, str]]:
+    """What is said of every problem, and the package of the module that says it."""
+    modules = [import_module(name) for name in _modules() if name.endswith(".about")]
+    found = ((value, module) for module in modules for value in vars(module).values())
+    return {value.name: (value, module.__package__) for value, module in found if isinstance(value, About)}
+
+
 def problems() -> dict[str, Problem]:
-    """Every problem by name: the classes with an attribute ``about`` of all modules. Needs dolfinx.
+    """Every problem by name. Needs dolfinx.
 
     Raises:
         TypeError: If nothing solves a problem of which something is said.
     """
-    classes = [
-        value
-        for module in map(import_module, _modules())
-        for value in vars(module).values()
-        if isinstance(value, type) and "about" in vars(value) and value.__module__ == module.__name__
-    ]
-    by_name = {cls.about.name: cls for cls in classes}
-    unsolved = [name for name in abouts() if name not in by_name]
-    if unsolved:
-        raise TypeError(f"no class has about = About({unsolved[0]!r}, ...)")
-    return {name: by_name[name]() for name in abouts()}
+    return {name: _solver(name) for name in abouts()}
+
+
+@cache
+def _solver(name: str) -> Problem:
+    """The problem of that name; only modules in the folder in which something is said of it are imported.
+
+    Raises:
+        TypeError: If no class there has it as its attribute ``about``.
+    """
+    about, package = _placed()[name]
+    for module in (import_module(each) for each in _modules() if each.startswith(f"{package}.")):
+        for value in vars(module).values():
+            if isinstance(value, type) and vars(value).get("about") is about:
+                return value()
+    raise TypeError(f"no class has about = About({name!r}, ...)")
 
 
 def get(name: str) -> Problem:
@@ -53,7 +63,7 @@ def get(name: str) -> Problem:
         raise InputError(f"unknown problem {name!r}; if it is a case: weakforms check {name}")
     if name not in abouts():
         raise InputError(f"unknown problem {name!r}{not_among(name, abouts(), 'the problems are')}")
-    return problems()[name]
+    return _solver(name)
 
 
 def symbol(name: str) -> str:

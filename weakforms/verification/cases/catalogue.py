@@ -8,7 +8,9 @@ from rich.console import Console
 from rich.table import Column, Table
 from rich.text import Text
 
+from weakforms.api import require_environment
 from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.problems.registry import abouts
 from weakforms.verification.cases import examples, references
 from weakforms.verification.cases.discovery import FoundCase, among, find_cases
 from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, scale_text
@@ -17,21 +19,15 @@ from weakforms.verification.crosscheck.verdicts import Verdicts
 from weakforms.verification.report.wording import plain_tex, plural, scientific, signed
 
 
-def _problems() -> dict[str, Any]:
-    from weakforms.api import require_environment
-
-    return require_environment().problems()
-
-
 def listing(paper: int | None = None) -> list[dict[str, Any]]:
     """One entry for each problem and case; without dolfinx, problems are left out."""
     entries = []
     try:
-        problems = _problems().values()
+        require_environment()
+        known = abouts().values()
     except EnvironmentLackError:
-        problems = ()
-    for problem in problems:
-        about = problem.about
+        known = ()
+    for about in known:
         if paper in (None, about.paper):
             entries.append({"kind": "problem", "id": about.name, "paper": about.paper, "title": about.title})
     for found in find_cases():
@@ -59,10 +55,10 @@ def describe(name: str) -> dict[str, Any]:
     for found in find_cases():
         if found.id == name:
             return _case_facts(found)
-    problems = _problems()
-    if name in problems:
-        return _problem_facts(problems[name])
-    known = [*problems, *(found.id for found in find_cases())]
+    registry = require_environment()
+    if name in abouts():
+        return _problem_facts(registry.get(name))
+    known = [*abouts(), *(found.id for found in find_cases())]
     raise InputError(f"unknown problem or case {name!r}; {among(name, known)}")
 
 
