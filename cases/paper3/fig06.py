@@ -12,12 +12,12 @@ from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Soluti
 
 TUBES = {
     length: fluid_tube(L=length, delta=2, secondary=True).on(
-        secondary_cells=48, secondary_step=step, secondary_end=end
+        secondary_cells=48, secondary_around=around, secondary_step=step, secondary_end=end
     )
-    for length, end, step in ((24, 0.96, 0.25), (8, 0.92, 0.18))
+    for length, around, end, step in ((24, 24, 0.96, 0.25), (8, 32, 0.92, 0.18))
 }
-"""On twice as many cells as by default, which resolve the foot of the bulge, and just past the states drawn
-in figures 6 and 8. The steps are long, because no branch is drawn."""
+"""On twice as many cells along the tube as by default, which resolve the foot of the bulge, and just past the
+states drawn in figures 6 and 8. The steps are long, because no branch is drawn."""
 TABLES = {24: "fig06", 8: "fig06_L_8"}
 BENT = At("zw", 7.779, branch="secondary", profile=())
 MERIDIANS = {0: r"$\Theta = 0$", 90: r"$\Theta = \pi/2$", 180: r"$\Theta = \pi$"}

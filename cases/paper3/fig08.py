@@ -21,12 +21,13 @@ from weakforms.cases import (
 
 SHORT, LONG = (
     fluid_tube(L=length, delta=2, secondary=True).on(
-        secondary_cells=48, secondary_step=step, secondary_end=end
+        secondary_cells=48, secondary_around=around, secondary_step=step, secondary_end=end
     )
-    for length, end, step in ((8, 0.92, 0.18), (24, 0.96, 0.25))
+    for length, around, end, step in ((8, 32, 0.92, 0.18), (24, 24, 0.96, 0.25))
 )
-"""On twice as many cells as by default, which resolve the foot of the bulge (Z = 0.93, Theta = 0), and just
-past the states drawn in figures 6 and 8. The steps are long, because no branch is drawn."""
+"""On twice as many cells along the tube as by default, which resolve the foot of the bulge (Z = 0.93,
+Theta = 0), and just past the states drawn in figures 6 and 8. The steps are long, because no branch is
+drawn."""
 SHOWN = {
     "a": (SHORT, At("zw", 7.336, branch="secondary", profile=()), 8, "z_w = 7.336"),
     "b": (LONG, At("zw", 7.779, branch="secondary", profile=()), 24, "z_w = 7.779"),
