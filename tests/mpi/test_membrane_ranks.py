@@ -41,6 +41,7 @@ def test_adapted_meshes(same_on_ranks):
     assert square[1] == 4 * square[0] > 4 * 64
 
 
+@pytest.mark.slow
 def test_moved_supports(same_on_ranks, tmp_path):
     """A ring of a file whose inner edge is turned and raised."""
     sides, rows = 12, 4

@@ -16,6 +16,7 @@ def test_tube(same_on_ranks):
 
 
 @pytest.mark.paper2
+@pytest.mark.slow
 def test_lines_in_two_parameters(same_on_ranks):
     plane = {"problem": "diagram", "alpha": 0.0, "high": 1.2, "u_end": 2.7}
     (found,) = same_on_ranks([plane | {"numerics": {"cells": 48, "levels": 2}}])
@@ -30,6 +31,7 @@ def test_lines_of_bending(same_on_ranks):
     assert [point.kind for point in found.special_points].count("fold_n1") == 2
 
 
+@pytest.mark.slow
 def test_lines_of_balloons_parts_of_them_and_long_tubes(same_on_ranks):
     tube = {"body": "infinite_tube", "ends": "held", "kind": "localisation,n1", "high": 1.2}
     balloon = {"body": "sphere", "x": "alpha", "kind": "fold", "low": 0.2}
@@ -88,6 +90,7 @@ def test_whole_tube_and_eigenvalues(same_on_ranks):
 
 
 @pytest.mark.paper2
+@pytest.mark.slow
 def test_lopsided_states_of_a_tube(same_on_ranks):
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.4, "extent": "full", "secondary": True}
     relaxed = whole | {"energy": "relaxed"}
@@ -122,6 +125,7 @@ def test_wrinkled_tubes(same_on_ranks):
 
 
 @pytest.mark.paper2
+@pytest.mark.slow
 def test_early_wrinkles(same_on_ranks):
     numerics = MESH | {"cells": 48, "degree": 6, "step": 0.2}
     far = {"problem": "tube", "energy": "relaxed", "contact": "frictionless", "numerics": numerics}
@@ -139,6 +143,7 @@ def test_early_wrinkles(same_on_ranks):
 
 
 @pytest.mark.paper2
+@pytest.mark.slow
 def test_a_bent_tube_that_wrinkles(same_on_ranks):
     surface = {"secondary_cells": 8, "secondary_around": 4, "secondary_degree": 3}
     bent = {"problem": "tube", "alpha": 0, "lf": 10, "u_end": 1.1, "secondary": True, "secondary_n": 1}
@@ -149,6 +154,7 @@ def test_a_bent_tube_that_wrinkles(same_on_ranks):
 
 
 @pytest.mark.paper2
+@pytest.mark.slow
 def test_states_of_an_uneven_tube(same_on_ranks):
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.6, "extent": "full", "secondary": True}
     (found,) = same_on_ranks([whole | {"uneven": 0.01, "numerics": MESH}])
@@ -166,6 +172,7 @@ def test_tube_with_waves_around(same_on_ranks):
 
 
 @pytest.mark.paper2
+@pytest.mark.slow
 def test_tube_whose_spring_lets_go(same_on_ranks):
     pushing = {"problem": "tube", "contact": "adhesive", "phase": "deflation", "spring": "unilateral"}
     same_on_ranks([pushing | {"delta1": 2.0, "at": [("p", 2.0), ("p", 0.5)], "numerics": MESH}])

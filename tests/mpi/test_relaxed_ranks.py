@@ -18,12 +18,14 @@ def test_waves_around_the_cylinder(same_on_ranks):
     same_on_ranks([fluid | {"numerics": MESH}])
 
 
+@pytest.mark.slow
 def test_waves_around_the_hemisphere(same_on_ranks):
     low = {"problem": "hemisphere", "n": [1], "low_end": -0.82, "at": [("zw", -0.8)]}
     mesh = {"cells": 4, "levels": 2, "step": 0.2}
     same_on_ranks([low | {"numerics": mesh}])
 
 
+@pytest.mark.slow
 def test_real_wave_numbers(same_on_ranks):
     mesh = {"cells": 4, "levels": 2}
     linear = {"problem": "wrinkled_linear", "zw": 4.0}

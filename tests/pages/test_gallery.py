@@ -118,6 +118,7 @@ def test_bending_comes_before_the_limit_point(tmp_path):
     assert min(numbers(text, "bifurcation_point at zw =")) < limit
 
 
+@pytest.mark.slow
 def test_long_tubes_bend_before_their_limit_point(tmp_path):
     text = ran("bending_lines", tmp_path)
     one, two = numbers(text, r"fold_n1 on the line \w+: lf =")

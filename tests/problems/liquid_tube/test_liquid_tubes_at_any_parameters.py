@@ -87,6 +87,7 @@ def test_a_liquid_tube_near_the_limit_of_its_law_ends_under_a_hundredfold_pressu
     assert last == pytest.approx(100 * 1.784 / 2 / 0.6225, rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_bent_branch_whose_level_hardly_falls_ends_where_it_is_bent_very_far():
     """The law stiffens: the level stayed near 18, and 300 s were not enough for the branch."""
     given = {"L": 2.058, "delta": 4.855, "gamma": 1.18, "alpha": 0.4226, "n_max": 1, "secondary": True}

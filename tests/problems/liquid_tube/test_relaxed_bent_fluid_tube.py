@@ -40,6 +40,7 @@ def values(energy, index):
     return {name: q.value for name, q in solved(energy).states[index].quantities.items()}
 
 
+@pytest.mark.slow
 def test_a_taut_state_and_the_bifurcation_are_those_of_the_law():
     ours, theirs = (values(energy, 0) for energy in ("relaxed", "standard"))
     assert ours.keys() - {"wrinkled_fraction"} == theirs.keys()

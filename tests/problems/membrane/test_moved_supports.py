@@ -75,6 +75,7 @@ def test_a_ring_that_rises_is_one_whose_rim_sinks(ring):
     assert up["V"] - down["V"] == pytest.approx(0.3 * 1.1**2 * np.pi * (1 - 0.4**2), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_sheet_that_is_turned_as_a_whole_has_the_same_energy(ring):
     (one, other) = (
         numbers(solve("membrane", mesh=ring, **GIVEN | more))

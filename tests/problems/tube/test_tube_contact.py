@@ -136,6 +136,7 @@ def test_a_patch_that_grows_far_beyond_the_frictionless_one_has_its_history(chan
         assert point.monitors["line_force"] < 1e-3
 
 
+@pytest.mark.slow
 def test_the_first_patch_against_a_stiff_spring_is_found_by_way_of_soft_ones():
     """Newton's method led from the free membrane to stretches beyond the longest chain."""
     law = Chosen("three_chain", (("nkt", 0.3411), ("links", 368.7)))

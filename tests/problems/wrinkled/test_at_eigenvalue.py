@@ -30,6 +30,7 @@ def test_a_state_is_solved_for_at_the_value_of_an_eigenvalue():
     assert same["V"].value == pytest.approx(state.quantities["V"].value, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_an_eigenvalue_that_jumps_over_a_value_has_no_state_there():
     """Where the taut zone opens at ``zw = 5.079``, the lowest eigenvalue jumps from 0.185 to 0.264."""
     result = with_states("wrinkled_tube", TUBE | {"n": [2]}, ("Lambda_n2_1", 0.22, "all"))

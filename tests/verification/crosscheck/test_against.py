@@ -128,6 +128,7 @@ def another():
     return {n: [float(s.quantities[n].value) for s in result.states] for n in ("u_max", "p", "V")}
 
 
+@pytest.mark.slow
 def test_a_wrong_parameter_is_named_with_its_size(another):
     found = compare("tube", another, against=TUBE, over="u_max", accuracy=1e-6, cause=True)
     assert [v.causes[0] for v in found.verdicts] == ["equals alpha 0.5 % too large"] * 2
