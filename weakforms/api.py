@@ -26,6 +26,7 @@ def require_environment() -> Any:
 
         # This comes first: a .petscrc in the current folder, written by anybody, could load a library.
         petsc4py.init(["weakforms", "-skip_petscrc"], comm=world())
+        # The base of most problems imports every library that a solve needs; problems come when asked for.
         from weakforms.problems import branch_problem, registry  # noqa: F401
     except ImportError as error:
         missing = (error.name or str(error)).partition(".")[0]

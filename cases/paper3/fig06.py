@@ -17,7 +17,8 @@ TUBES = {
     for length, around, end, step in ((24, 24, 0.96, 0.25), (8, 32, 0.92, 0.18))
 }
 """On twice as many cells along the tube as by default, which resolve the foot of the bulge, and just past the
-states drawn in figures 6 and 8. The steps are long, because no branch is drawn."""
+states drawn in figures 6 and 8, which share these solutions. The steps are long, because no branch is drawn.
+Around the long tube 24 cells are enough; the short one needs 32 for a state of figure 8."""
 TABLES = {24: "fig06", 8: "fig06_L_8"}
 BENT = At("zw", 7.779, branch="secondary", profile=())
 MERIDIANS = {0: r"$\Theta = 0$", 90: r"$\Theta = \pi/2$", 180: r"$\Theta = \pi$"}
