@@ -30,12 +30,9 @@ signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 
 CASE = re.compile(r"test_cases\.py::\w+\[([^]:]+)")
 RANKS = "tests/mpi"
-"""Several ranks each: one of them at a time."""
-BEHIND = 10
-"""How much lower the priority of all other tests is (``nice``). Ranks wait for one another at every step; if
-they have to wait for a core too, they take longer: two ranks beside one other process take 3.2 s at 10 and
-4.3 s at 5 for what takes them 3.1 s alone."""
-LONG = (RANKS, "paper3.secondary", "paper3.fig06")
+"""Two ranks each: one worker runs all of them, and they come last. Ranks wait for one another at every step;
+they are alone then, and most of their forms are compiled."""
+LONG = ("paper3.secondary", "paper3.fig06")
 """What takes minutes begins first, so that no worker is left to be waited for."""
 SILENCE = 60.0
 """Seconds after which a log shows how far the tests are."""
@@ -80,6 +77,8 @@ def pytest_xdist_make_scheduler(config, log):
             for scope in reversed(long):
                 if scope in self.workqueue:
                     self.workqueue.move_to_end(scope, last=False)
+            if RANKS in self.workqueue:
+                self.workqueue.move_to_end(RANKS)
             super()._assign_work_unit(node)
 
         def remove_node(self, node):
@@ -92,13 +91,6 @@ def pytest_xdist_make_scheduler(config, log):
             return crashed
 
     return CasesAndFiles(config, log) if config.getoption("dist") == "loadscope" else None
-
-
-def pytest_runtest_setup(item) -> None:
-    """Let tests on several ranks, which come first, go before the others."""
-    parallel = hasattr(item.config, "workerinput")
-    if parallel and not item.nodeid.startswith(f"{RANKS}/") and os.nice(0) < BEHIND:
-        os.nice(BEHIND)
 
 
 def pytest_collection_finish(session) -> None:

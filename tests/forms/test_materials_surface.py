@@ -245,6 +245,7 @@ def test_the_relaxed_energy_by_the_metric_is_the_state_table(model):
             assert np.diag(turned) == pytest.approx([wanted[1] / (2 * a), wanted[2] / (2 * b)], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_hemisphere_of_gents_rubber_that_hardly_stiffens_is_the_papers():
     """With a large limit Gent's law gives the neo-Hookean results."""
     found = [

@@ -5,6 +5,7 @@ import pytest
 pytestmark = pytest.mark.mpi
 
 
+@pytest.mark.slow
 def test_annulus(same_on_ranks):
     coarse = {"cells": 16, "levels": 2, "step": 0.3}
     turned = {"problem": "annulus", "psi_end": 0.2, "numerics": coarse, "at": [("psi", 0.1)]}
@@ -29,6 +30,7 @@ def test_torus(same_on_ranks):
     assert [point.kind for point in found.special_points] == ["limit_point"]
 
 
+@pytest.mark.slow
 def test_waves_around_a_torus(same_on_ranks):
     given = {"problem": "torus", "alpha": 0.0, "v_end": 3.8, "n": (0, 1), "at": [("v", 2.0)]}
     (found,) = same_on_ranks([given | {"numerics": {"cells": 16, "levels": 2, "step": 0.3}}])

@@ -5,6 +5,7 @@ import pytest
 pytestmark = [pytest.mark.mpi]
 
 
+@pytest.mark.slow
 def test_other_laws(same_on_ranks):
     tube = {"problem": "fluid_tube", "model": "ogden", "n_max": 1, "zw_end": 0.97}
     tube |= {"at": [("zw", 5.4), ("r_mid", 1.0)], "numerics": {"cells": 24, "levels": 2, "step": 1}}

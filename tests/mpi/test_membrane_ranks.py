@@ -31,6 +31,7 @@ def test_membrane(same_on_ranks):
     assert [len(result.special_points) for result in found] == [1, 0, 0, 2, 1, 0]
 
 
+@pytest.mark.slow
 def test_adapted_meshes(same_on_ranks):
     """The triangles that are cut are the same on any number of ranks, by symmetry and by value."""
     coarse = {"cells": 4, "levels": 2, "degree": 1}

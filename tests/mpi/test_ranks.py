@@ -24,6 +24,7 @@ def test_lines_in_two_parameters(same_on_ranks):
     assert [point.kind for point in found.special_points] == ["wrinkling_mirror", "tip_mirror"]
 
 
+@pytest.mark.slow
 @pytest.mark.paper2
 def test_lines_of_bending(same_on_ranks):
     plane = {"problem": "diagram", "alpha": 0.0, "x": "lf", "kind": "fold,n1", "low": 7.0, "high": 8.0}
@@ -72,6 +73,7 @@ def test_lines_of_wrinkled_tubes_filled_in_part(same_on_ranks):
     assert "fold" in {branch.name for branch in found.branches}
 
 
+@pytest.mark.slow
 @pytest.mark.paper2
 def test_controls_of_inflation(same_on_ranks):
     inflated = {"problem": "controls", "alpha": 0.0, "V_r": 20.0, "numerics": MESH | {"cells": 24}}
@@ -162,6 +164,7 @@ def test_states_of_an_uneven_tube(same_on_ranks):
     assert kinds[:2] == ["limit_point", "volume_fold"]
 
 
+@pytest.mark.slow
 @pytest.mark.paper2
 def test_tube_with_waves_around(same_on_ranks):
     half = {"problem": "tube", "alpha": 0, "u_end": 1.6, "n": [0, 2], "at": [("u_max", 1.2)]}

@@ -128,6 +128,7 @@ def test_long_tubes_bend_before_their_limit_point(tmp_path):
     assert "lf = 8: bends first" in text
 
 
+@pytest.mark.slow
 def test_a_held_tube_bends_and_bulges_at_once_where_a_closed_one_has_its_limit(tmp_path):
     text = ran("long_tubes", tmp_path, str(tmp_path / "pears.svg"))
     lam1, p = (numbers(text, rf"{name} =") for name in ("lam1", "p"))
@@ -208,6 +209,7 @@ def test_a_notebook_runs_from_cell_to_cell(name, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_the_plane_of_tubes(tmp_path):
     said = ran("diagram", tmp_path)
     table = references.load("beyond", "lines_cusp_alpha")

@@ -17,7 +17,9 @@ AS_OGDEN = {
     [
         ("tube_scheme", {"p_end": 1.9}, {"cells": 32, "steps": 4}),
         ("circular_scheme", {}, {"cells": 32, "steps": 4}),
-        ("fluid_tube_surface", {"extent": "half"}, {"cells": 4, "degree": 3}),
+        pytest.param(
+            "fluid_tube_surface", {"extent": "half"}, {"cells": 4, "degree": 3}, marks=pytest.mark.slow
+        ),
     ],
 )
 def test_the_law_of_mooney_and_rivlin_by_two_names_gives_the_same_numbers(problem, given, numerics):

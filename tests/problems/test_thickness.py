@@ -129,8 +129,11 @@ def numbers(
     [
         ("circular", {"M": 0.5, "beta": 1.25, "t_end": 0.6}, "0.5 + X", ("t0", 0.5)),
         ("circular", {"t_end": 0.6}, "1", ("t0", 0.5)),
-        ("wrinkled_tube", {"M": 0.5, "load_end": 3.0, "n": [5]}, "0.5 + Z/L", ("zw", 2.5)),
-        ("hemisphere", {"low_end": -0.8, "n": [5]}, "1", ("zw", -0.7)),
+        pytest.param(
+            *("wrinkled_tube", {"M": 0.5, "load_end": 3.0, "n": [5]}, "0.5 + Z/L", ("zw", 2.5)),
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(*("hemisphere", {"low_end": -0.8, "n": [5]}, "1", ("zw", -0.7)), marks=pytest.mark.slow),
     ],
 )
 def test_the_expression_of_a_built_in_thickness_gives_its_numbers(problem, built_in, text, at):

@@ -53,6 +53,7 @@ def test_the_mesh_follows_the_front(stretched):
     assert state.quantities["f_w"].value == pytest.approx(share, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_the_torque_has_twice_the_order_of_the_elements_although_a_front_is_inside():
     runs = [
         solve(

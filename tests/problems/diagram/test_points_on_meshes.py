@@ -16,6 +16,7 @@ def onsets(**given):
     return found.points("wrinkling_n1")
 
 
+@pytest.mark.slow
 def test_a_point_outside_of_the_window_on_the_coarsest_mesh_is_found():
     """On 8 cells the least resultant is too small by 0.04: the tube is wrinkled at ``lf = 7`` already."""
     (point,) = onsets(low=7.0, high=8.5, numerics={"degree": 3, "cells": 32, "step": 0.3})
@@ -48,6 +49,7 @@ def test_a_window_with_its_margin():
         assert window.outside(inside | {name: beyond}, "u_max") == [(name, side)]
 
 
+@pytest.mark.slow
 def test_a_point_located_by_a_resultant_has_the_order_of_the_resultant():
     """``delta1`` turns near the second onset, so that its last difference is small by accident."""
     given = {"kind": "mirror", "alpha": 0.0, "lf": 5.60665696579963, "u_end": 3.0}

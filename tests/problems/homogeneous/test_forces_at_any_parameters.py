@@ -32,6 +32,7 @@ def test_a_tube_under_a_large_force_begins_as_a_strip_in_tension(force):
     assert 2 * (lam - lam**-2) * (1 + alpha / lam) == pytest.approx(force, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_stiffening_tube_under_a_force_is_not_turned_inside_out():
     given = {"model": "three_chain", "force": 55.43, "nkt": 0.9659, "links": 209600.0}
     columns = solve("infinite_tube", **given, lam_end=1.05).branches[0].columns

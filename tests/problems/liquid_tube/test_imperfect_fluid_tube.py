@@ -81,6 +81,7 @@ def test_the_force_of_a_tilt_is_that_of_the_meridian(about, even):
     assert expanded(even, "tilt").push == pytest.approx(force, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_an_opposite_tilt_bends_to_the_opposite_side():
     one, other = (solve(NAME, tilt=tilt, v_start=0.9, u_end=0.3, numerics=COARSE) for tilt in (0.1, -0.1))
     for kind in ("limit_point", "volume_fold"):
@@ -104,6 +105,7 @@ def test_detached_states_of_an_uneven_tube_have_a_smallest_volume():
     assert natural_side < 0 < detached_side
 
 
+@pytest.mark.slow
 def test_forces_of_tilt_and_thickness_add_up(even):
     """A tube that is tilted and uneven has nearly the limit of one whose tilt has the same force."""
     tilt, forces = 0.05, {name: expanded(even, name).push for name in IMPERFECTIONS}

@@ -75,6 +75,7 @@ def test_branches_without_limit_point_or_bifurcation_have_no_coincidence():
         coincidence._Finder._points(None, path)
 
 
+@pytest.mark.slow
 def test_a_liquid_tube_near_the_limit_of_its_law_ends_under_a_hundredfold_pressure():
     """The residual of its stiff equations was above the limit; then its level rose without end."""
     law = {"model": "gent", "shear": 1.784, "jm": 89.3}
@@ -119,6 +120,7 @@ def test_a_stiffening_liquid_tube_ends_where_it_is_wide():
     assert np.sqrt(columns["V"][-1] / (np.pi * 3.331)) == pytest.approx(10, rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_bent_state_that_is_far_is_reached_by_steps():
     """Newton's method with the whole amplitude at once diverges there."""
     given = {

@@ -55,6 +55,7 @@ def test_a_taut_state_and_the_bifurcation_are_those_of_the_law():
         assert begins[0].values[name] == pytest.approx(begins[1].values[name], rel=1e-7)
 
 
+@pytest.mark.slow
 def test_a_wrinkled_state_has_no_negative_resultant_and_holds_less():
     ours, theirs = (values(energy, 1) for energy in ("relaxed", "standard"))
     assert theirs["T_min"] < -0.05

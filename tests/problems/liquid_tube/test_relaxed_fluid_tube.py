@@ -73,6 +73,7 @@ def test_a_first_integral_is_constant_across_the_fronts():
     assert np.ptp(field.columns["H"]) < min(field.uncertainty["H"], 1e-3)
 
 
+@pytest.mark.slow
 def test_a_volume_that_it_does_not_have_is_refused_with_the_range():
     with pytest.raises(InputError, match=r"V = 1000 is not taken .* V ranges over \[0, 38"):
         solved("relaxed", ("V", 1000.0))

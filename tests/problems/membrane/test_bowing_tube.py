@@ -25,6 +25,7 @@ def test_a_quarter_of_a_tube(degree):
     assert lengths == pytest.approx({"held": chord, "Y": 2 * 3.0, "Z": chord})
 
 
+@pytest.mark.slow
 def test_an_even_tube_bows_where_tube_does():
     """One bifurcation, of one wave, by the axisymmetric problem with waves around."""
     own = solve("membrane", mesh="tube", lf=10, delta=1, alpha=0.0, w_end=0.7, numerics=COARSE)

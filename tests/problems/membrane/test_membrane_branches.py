@@ -184,6 +184,7 @@ def test_a_quarter_has_the_numbers_of_the_whole(tmp_path):
         assert copies * own.value == pytest.approx(other.value, rel=3e-5), name
 
 
+@pytest.mark.slow
 def test_work_of_gas_is_the_change_of_strain_energy(tmp_path):
     """DU = p dV on a mesh without any symmetry, with a held hole."""
     path = shapes.written(tmp_path / "hole.msh", lambda: shapes.round_sheet(True), 0.4)
@@ -204,6 +205,7 @@ def test_the_order_of_a_file_does_not_matter(tmp_path):
     assert other.points[other.centre] == pytest.approx(given.points[given.centre])
 
 
+@pytest.mark.slow
 def test_an_ell_rises_most_near_its_inner_corner(tmp_path):
     path = shapes.written(tmp_path / "ell.msh", shapes.ell, 0.25)
     found = weakforms.solve("membrane", mesh=str(path), w_end=0.4, at={"w_max": 0.3}, numerics={"levels": 2})

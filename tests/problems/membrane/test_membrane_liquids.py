@@ -141,6 +141,7 @@ def test_a_flat_sheet_ponds_at_the_closed_form(of, square_of_wave):
             assert factor.negative_count() == count
 
 
+@pytest.mark.slow
 def test_the_square_under_a_liquid_is_that_of_rectangle():
     """The same triangles by another model, without its symmetry: the same numbers and points to round-off."""
     given = {"alpha": 0.0, "gamma": 5.0, "w_end": 0.9, "at": {"w_c": 0.5}, "numerics": COARSE}
@@ -179,6 +180,7 @@ def test_gas_of_a_given_volume_stays_stable_past_the_limit_pressure():
     assert not branch["n_held"].any()
 
 
+@pytest.mark.slow
 def test_a_bowl_of_a_file_holds_the_liquid_on_its_upper_side(tmp_path):
     """Whatever the orientation in the file, and wherever the surface lies."""
     of = bowl()

@@ -36,6 +36,7 @@ def test_a_disk_of_radial_thickness_is_that_of_circular():
         assert own.quantities[name].value == pytest.approx(value, rel=5e-5), name
 
 
+@pytest.mark.slow
 def test_twice_the_thickness_bears_twice_the_load():
     given = {"alpha": 0.1, "w_end": 0.31, "at": {"w_c": 0.3}, "numerics": {"cells": 4, "levels": 2}}
     (once,), (twice,) = (solve("membrane", thickness=text, **given).states for text in (None, "2"))

@@ -54,6 +54,7 @@ def test_edges_that_are_moved_are_where_the_motion_has_them(tmp_path, degree):
     assert after[~hole] == pytest.approx(rest[~hole], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_turned_ring_has_the_energy_of_the_annulus(ring):
     """With little gas, against the problem of a plane: a taut ring, its inner edge turned by ten degrees."""
     given = {"alpha": 0.1, "w_end": 0.31, "numerics": {"levels": 2, "p_start": 1e-3}}
@@ -66,6 +67,7 @@ def test_a_turned_ring_has_the_energy_of_the_annulus(ring):
     assert branch["f_w"][0] == 0
 
 
+@pytest.mark.slow
 def test_a_ring_that_rises_is_one_whose_rim_sinks(ring):
     up, down = (
         numbers(solve("membrane", mesh=ring, moved=name, shift_z=shift, **GIVEN))

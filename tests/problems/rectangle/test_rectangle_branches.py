@@ -210,6 +210,7 @@ def test_the_sheet_of_a_state_is_whole_and_faces_upwards():
     assert (triangles["state"] == 1).all()
 
 
+@pytest.mark.slow
 def test_a_law_without_stress_at_a_place_is_an_error_that_says_so():
     with pytest.raises(ConvergenceError, match="lower w_end"):
         solve(

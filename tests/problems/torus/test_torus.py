@@ -78,6 +78,7 @@ def test_a_law_that_locks_ends_the_branch():
     assert found.failures == []
 
 
+@pytest.mark.slow
 def test_the_pressure_is_in_proportion_to_the_stiffness_of_the_law():
     given = {"b": 0.3, "v_end": 1.5, "numerics": COARSE | {"step": 0.3}, "at": {"r_out": 1.32}}
     stiff, soft = (

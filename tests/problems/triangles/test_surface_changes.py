@@ -7,6 +7,7 @@ from weakforms import solve
 pytestmark = pytest.mark.paper5
 
 
+@pytest.mark.slow
 def test_eigenvalues_beside_a_change_err_by_what_is_left_of_the_bracket():
     """They are those at its ends, and pass through zero somewhere between."""
     mesh = {"meridional": 60, "circumferential": 48, "load_start": 5.0, "load_end": 5.3}

@@ -160,6 +160,7 @@ def test_classes_of_a_round_tube_are_families_of_waves(families, branch, paritie
     assert found == pytest.approx(min(each), rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_tube_that_bends_after_it_could_be_oval_has_an_oval_mode_of_each_class():
     """The counts are those of the ordinary tube: one of n = 2, even, whose sine and cosine part."""
     given = {"delta1": 2.0, "lf": 3.0, "u_end": 1.3, "n": (0, 2)}

@@ -168,6 +168,7 @@ def test_without_wave_numbers_nothing_changes():
     assert one["p"] == pytest.approx(other["p"], abs=1e-10)
 
 
+@pytest.mark.slow
 def test_another_law_bends_too():
     result = solve("tube", model="ogden", lf=10.0, u_end=1.2, n=(1,), numerics=LONG_STEPS)
     assert result.special_points[0].kind in ("bifurcation_n1", "limit_point")

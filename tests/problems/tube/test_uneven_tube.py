@@ -21,6 +21,7 @@ def both_sides():
     return [solve("tube", uneven=uneven, **WHOLE, numerics=COARSE) for uneven in (1e-3, -1e-3)]
 
 
+@pytest.mark.slow
 def test_the_detached_branch_has_a_largest_pressure_and_a_smallest_volume(both_sides):
     for found in both_sides:
         assert found.failures == []

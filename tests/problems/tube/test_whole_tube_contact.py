@@ -12,9 +12,11 @@ from weakforms.problems.tube.phases import TubePhases
 pytestmark = pytest.mark.paper2
 PHASES = (
     {"contact": "frictionless"},
-    {"contact": "adhesive"},
+    pytest.param({"contact": "adhesive"}, marks=pytest.mark.slow),
     {"contact": "adhesive", "phase": "deflation"},
-    {"contact": "adhesive", "phase": "deflation", "spring": "unilateral"},
+    pytest.param(
+        {"contact": "adhesive", "phase": "deflation", "spring": "unilateral"}, marks=pytest.mark.slow
+    ),
 )
 
 

@@ -17,6 +17,7 @@ def with_states(problem, given, *wanted):
     return solve_requests(problem, rest, given["numerics"], requests, branch_uncertainty=False)
 
 
+@pytest.mark.slow
 def test_a_state_is_solved_for_at_the_value_of_an_eigenvalue():
     result = with_states("wrinkled_tube", TUBE | {"n": [2]}, ("Lambda_n2_2", 0.3))
     (state,) = result.states
