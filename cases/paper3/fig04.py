@@ -12,8 +12,8 @@ TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGT
 BENT = {key: fluid_tube(L=key[0], delta=2, secondary=True, **DENSITY[key[1]]) for key in TUBES}
 for gamma in (0.058, 0.232):
     BENT[24, gamma] = BENT[24, gamma].on(secondary_around=8)
-"""With half as many cells around as by default, which are enough for what is asked. No other figure has these two
-tubes."""
+"""With half as many cells around as by default, which are enough for what is asked: no other figure has these
+two tubes."""
 BENT_ASKED = {length: dict.fromkeys(("V", "r_mid", "r_mid_pi"), a) for length, a in ((8, 5e-7), (24, 1e-5))}
 
 
