@@ -40,6 +40,7 @@ def repeated(path, head: bytes, body: bytes, times: int, tail: bytes = b"") -> N
         stream.write(tail)
 
 
+@pytest.mark.slow
 def test_huge_files(tmp_path):
     whole = result_text()
     repeated(tmp_path / "rows.csv", b"u_max,p\n", b"1,2\n", 10_000_000)

@@ -152,7 +152,7 @@ resource.setrlimit(resource.RLIMIT_FSIZE, ({size}, {size}))
 """
 
 
-@pytest.mark.parametrize("size", [2000, 20_000])
+@pytest.mark.parametrize("size", [2000, pytest.param(20_000, marks=pytest.mark.slow)])
 def test_a_disk_that_is_full(tree, tmp_path, undisturbed, size):
     """The disk is full before the first solution, or before the report."""
     called = orderly(verify(tree, tmp_path, before=NO_FILE_ABOVE.format(size=size)).wait(), 2)

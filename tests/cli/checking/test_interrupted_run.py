@@ -71,7 +71,11 @@ def details(out) -> list[str]:
 
 @pytest.mark.parametrize(
     ("ending", "jobs", "status"),
-    [(signal.SIGINT, 1, 130), (signal.SIGKILL, 1, -signal.SIGKILL), (signal.SIGKILL, 2, -signal.SIGKILL)],
+    [
+        (signal.SIGINT, 1, 130),
+        pytest.param(signal.SIGKILL, 1, -signal.SIGKILL, marks=pytest.mark.slow),
+        (signal.SIGKILL, 2, -signal.SIGKILL),
+    ],
 )
 def test_an_interrupted_run_goes_on_where_it_was(weakforms, many, tmp_path, ending, jobs, status):
     start, out = starter(tmp_path), tmp_path / "out"

@@ -174,6 +174,7 @@ def test_a_solve_that_hangs_is_ended():
     assert 0.2 <= seconds < 10
 
 
+@pytest.mark.slow
 def test_time_spent_waiting_for_the_processor_does_not_count(monkeypatch):
     """A process that only waits is ended late, one that computes at the limit."""
     monkeypatch.setattr(runner, "WAITING", 15.0)  # a busy machine makes all of it slow

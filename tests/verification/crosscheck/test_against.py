@@ -178,12 +178,14 @@ DEAD = {
 grows, by scipy's boundary value solver."""
 
 
+@pytest.mark.slow
 def test_a_dead_load_is_named_where_stretches_vary():
     found = compare("tube", DEAD, against=TUBE, over="u_max", accuracy=1e-6, cause=True, only=["p"])
     assert found.verdicts[0].causes[0].startswith("is about the table times (1 + u_max)^1: a dead load")
     assert not any("lf" in text for text in found.verdicts[0].causes)
 
 
+@pytest.mark.slow
 def test_a_large_difference_of_a_parameter_is_named_with_its_size():
     """The tube is shorter by a tenth: its sensitivity alone says 13 %."""
     at = [("u_max", u) for u in np.linspace(0.3, 1.5, 7)]

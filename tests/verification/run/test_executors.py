@@ -132,6 +132,7 @@ def test_ranks_answer_a_batch_as_one_process_does(requests, tmp_path):
     assert energies(tmp_path / "there") == energies(tmp_path / "here")
 
 
+@pytest.mark.slow
 def test_ranks_check_a_case(tmp_path):
     """The ranks that solve must not wait for each other: rank 0 imports the solvers later than they do."""
     words = ["mpirun", "--oversubscribe", "-n", "3", sys.executable, "-m", "weakforms"]
