@@ -7,7 +7,6 @@ MESH = {"cells": 4, "levels": 2, "step": 1}
 PAPER = {"M": 1.5, "delta": 3, "Af": 0.4362}
 
 
-@pytest.mark.slow
 def test_waves_around_the_cylinder(same_on_ranks):
     fluid = {
         "problem": "wrinkled_tube",

@@ -5,7 +5,6 @@ import pytest
 pytestmark = [pytest.mark.mpi, pytest.mark.paper5]
 
 
-@pytest.mark.slow
 def test_surface(same_on_ranks):
     tube = {
         "problem": "surface",
