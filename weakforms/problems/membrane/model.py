@@ -143,7 +143,7 @@ class MembraneModel:
         self.direction = body.sign * body.reference.direction
         self._lifted = self._lift() if body.motion else []
         moved = sum(self._lifted, self.unknown)
-        self.deflection = ufl.dot(moved, ufl.as_vector(self.direction.tolist()))
+        self.deflection = ufl.dot(moved, fem.Constant(self.mesh, self.direction))
         self.membrane = self._at(self.unknown)
         self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
         self.area = comm.allreduce(fem.assemble_scalar(fem.form(ufl.as_ufl(1.0) * self.dx)), op=MPI.SUM)
@@ -164,7 +164,7 @@ class MembraneModel:
 
     def stretched(self) -> Expr:
         """The reference surface, stretched by ``delta``."""
-        middle = ufl.as_vector(self.body.reference.middle.tolist())
+        middle = fem.Constant(self.mesh, self.body.reference.middle)
         return middle + self.scalars["delta"][1] * (ufl.SpatialCoordinate(self.mesh) - middle)
 
     def _lift(self) -> list[Expr]:
@@ -193,7 +193,7 @@ class MembraneModel:
         start = self.stretched()
         given = (self.mesh, self.law, self.scalars, self.weight)
         position = start if displacement is None else sum(self._lifted, start + displacement)
-        edge, own = self.body.reference.edge, self.body.thickness
+        edge, own = fem.Constant(self.mesh, self.body.reference.edge), self.body.thickness
         up = fem.Constant(self.mesh, self.body.up) if self.body.tilt else None
         x, y, z = ufl.SpatialCoordinate(self.mesh)
         thick = own(x, {"Y": y, "Z": z}) if own else 1.0
@@ -203,17 +203,17 @@ class MembraneModel:
         at, start = self.membrane, self._at(None)
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         energy = (at.strain + at.load) * self.dx
-        mode = state(at.cauchy_green, self.law)
+        mode, area = state(at.cauchy_green, self.law), fem.Constant(self.mesh, self.area)
 
         def share(value: float) -> ufl.Form:
-            return ufl.conditional(ufl.eq(mode, value), 1.0, 0.0) / self.area * self.dx
+            return ufl.conditional(ufl.eq(mode, value), 1.0, 0.0) / area * self.dx
 
         reads = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2 * self.body.degree})
         given, slid = self.body.reference, {}
         if given.slides:
             inwards = given.points[given.centre] - given.points[given.far]
             inwards /= np.linalg.norm(inwards)
-            slid["u_far"] = ufl.dot(self.unknown, ufl.as_vector(inwards.tolist())) * self._at_node(given.far)
+            slid["u_far"] = ufl.dot(self.unknown, fem.Constant(self.mesh, inwards)) * self._at_node(given.far)
         return Formulation(
             unknown=self.unknown,
             residual=ufl.derivative(energy, self.unknown, test),
@@ -236,7 +236,7 @@ class MembraneModel:
         if self.body.load == "gas":  # the load's potential is -p times the volume
             return -ufl.diff(at.load - start.load, self.scalars["p"][1])
         zw = self.scalars["zw"][1]
-        over = depth(self.body.reference.edge, zw)
+        over = depth(fem.Constant(self.mesh, self.body.reference.edge), zw)
         return (depth(at.height, zw) - over) * at.flux + over * start.flux
 
     def _at_node(self, node: int) -> fem.Function:
@@ -248,7 +248,7 @@ class MembraneModel:
     def raised(self, height: float) -> np.ndarray:
         """Displacement in the direction of deflections by :attr:`Reference.rise` times a height."""
         rise = self._linear(self.body.reference.rise)
-        out = self._interpolated(ufl.as_vector((height * self.direction).tolist()) * rise)
+        out = self._interpolated(fem.Constant(self.mesh, height * self.direction) * rise)
         values = out.x.array[: self.system.size].copy()
         values[self.system.bc_dofs] = 0.0
         return values

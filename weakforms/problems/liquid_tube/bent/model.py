@@ -161,7 +161,7 @@ class SurfaceModel(MaterialSurface):
         energy = self.energy(self.unknown)
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         full_head = ufl.max_value(self.zw - self._fixed["L"], 0.0)
-        area = self.data.length * 2 * np.pi / self.copies
+        area = fem.Constant(self.mesh, self.data.length * 2 * np.pi / self.copies)
         # The fluxes of the disks are distributed over the surface, so that they are the integral of a form.
         base = ufl.pi * (self.zw - full_head) / area
         potential = -gamma * ufl.pi / 2 * (self.zw**2 - full_head**2) / area
@@ -192,7 +192,7 @@ class SurfaceModel(MaterialSurface):
     def _wrinkled_part(self, at: Surface) -> ufl.Form:
         """Part of the stress-free surface that is wrinkled."""
         wrinkled = ufl.lt(wrinkling_function(*principal_stretches(at)), 1)
-        share = self.copies / (2 * np.pi * self.data.length)
+        share = fem.Constant(self.mesh, self.copies / (2 * np.pi * self.data.length))
         rule = {"quadrature_degree": INDICATED * self.data.degree}
         return ufl.conditional(wrinkled, share, 0.0) * self._stretch * self.dx(metadata=rule)
 
