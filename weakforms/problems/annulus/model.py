@@ -19,6 +19,7 @@ from typing import Literal
 
 import numpy as np
 import ufl
+from dolfinx import fem
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
@@ -82,12 +83,14 @@ class AnnulusModel(MeridianModel):
         breaks = np.linspace(ring.a, 1.0, len(marks) + 1)
         mesh = Blocks(breaks, cells // len(marks), degree, 4 * degree, fronts)
         super().__init__(comm, body, {"psi": 0.0, "s": ring.s}, mesh, material=ring.law)
+        # Constants, with which rings of all sizes have the same code.
+        self._a, self._s = (fem.Constant(self.mesh, x) for x in (ring.a, ring.s))
         self.marks = Marks(marks, np.zeros(len(marks)))
         self.unknown.interpolate(lambda x: np.vstack([np.full_like(x[0], ring.s), np.zeros_like(x[0])]))
 
     def _uniform(self, at: Expr, q: Values) -> tuple[Expr, Expr]:
         """``(r/R, w)`` from which the unknowns are measured, so that their values at the edges are fixed."""
-        return q["s"] - self.ring.s, q["psi"] * (1 - at) / (1 - self.ring.a)
+        return q["s"] - self._s, q["psi"] * (1 - at) / (1 - self._a)
 
     def place(self) -> tuple[Expr, Expr]:
         """``R`` and its derivative in the mesh coordinate: geometric, since strains fall as ``1/R^2``."""
@@ -174,7 +177,7 @@ class AnnulusModel(MeridianModel):
             "U_edges": np.pi * edge * outer - np.pi * edge * inner,
             "M_in": -turn * moment * inner,
             "M_out": -turn * moment * outer,
-            "f_w": 2 / (1 - self.ring.a**2) * e["wrinkled"] * e["S"] * width * dx,
+            "f_w": 2 / (1 - self._a**2) * e["wrinkled"] * e["S"] * width * dx,
             "lam1_in": e["lam1"] * inner,
             "lam1_out": e["lam1"] * outer,
             "gw_in": e["gw"] * inner,

@@ -13,6 +13,7 @@ from dataclasses import replace
 from math import pi
 
 import ufl
+from dolfinx import fem
 from mpi4py import MPI
 
 from weakforms.problems.material_choice import Chosen
@@ -48,15 +49,16 @@ class TorusModel(MeridianModel):
             name=self.name,
             parameters=(),
             length=lambda _q: pi,
-            radius=lambda t, _q: 1 + b * ufl.cos(t),
-            thickness=lambda _t, _q: b,
-            shape=lambda t, _q: (1.0, b * ufl.sin(t)),
+            radius=lambda t, _q: 1 + self._b * ufl.cos(t),
+            thickness=lambda _t, _q: self._b,
+            shape=lambda t, _q: (1.0, self._b * ufl.sin(t)),
             held=((None, 0.0), (None, 0.0)),
-            scales=lambda _q: (1 / b, 1.0),
+            scales=lambda _q: (1 / self._b, 1.0),
         )
-        self.stress_free = stress_free_volume(b)
         mesh = Blocks([0.0, pi], cells, degree, 4 * degree)
         super().__init__(comm, body, {"p": 0.0}, mesh, material=law)
+        # Constants, with which tori of all sizes have the same code.
+        self._b, self._stress_free = (fem.Constant(self.mesh, x) for x in (b, stress_free_volume(b)))
 
     def formulation(self) -> Formulation:
         r"""The weak form with the columns of the whole torus.
@@ -68,7 +70,7 @@ class TorusModel(MeridianModel):
         dt, whole = self.dx, WHOLE * e["width"]
         monitors = {
             "V": whole * e["volume"] * dt,
-            "v": whole / self.stress_free * e["volume"] * dt,
+            "v": whole / self._stress_free * e["volume"] * dt,
             "Pi": whole * self.potential * dt,
             "U": whole * self.strain * dt,
             "virial": whole * e["weight"] * (t1 + t2) * e["lam1"] * e["lam2"] * dt,
