@@ -110,4 +110,5 @@ CASE = Case(
         ),
     ),
     asked={"T_x": 1e-3, "M": 1e-3, "f_w": 0.2},
+    slow=True,
 )

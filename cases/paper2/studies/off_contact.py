@@ -48,4 +48,5 @@ CASE = Case(
     ),
     asked=ASKED,
     quick=True,
+    slow=True,
 )

@@ -64,6 +64,7 @@ def test_a_wrinkled_state_has_no_negative_resultant_and_holds_less():
     assert theirs["V"] - 2e-2 < ours["V"] < theirs["V"] - 1e-3
 
 
+@pytest.mark.slow
 def test_a_branch_has_how_much_is_wrinkled():
     part = solved("relaxed").branch("secondary").columns["wrinkled_fraction"]
     assert part[0] == 0
