@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
+from weakforms.solvers.support import memory
 from weakforms.solvers.support.memory import release
 
 PAGE, PIECE, COUNT = 4096, 100_000, 2000
@@ -23,3 +24,15 @@ def test_memory_that_is_freed_between_pieces_in_use_is_given_back():
     release(MPI.COMM_SELF)
     assert resident() < full - COUNT * PIECE / 2
     assert last.all()
+
+
+def test_a_small_solve_is_not_followed_by_a_search_for_garbage(monkeypatch):
+    release(MPI.COMM_SELF)
+    searches = []
+    monkeypatch.setattr(memory.gc, "collect", lambda: searches.append(True))
+    release(MPI.COMM_SELF)
+    assert not searches
+    grown = np.ones(2 * memory.GROWTH, dtype=np.uint8)
+    release(MPI.COMM_SELF)
+    assert searches
+    assert grown.all()

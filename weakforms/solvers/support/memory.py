@@ -12,11 +12,21 @@ from __future__ import annotations
 
 import ctypes
 import gc
+import resource
 from contextlib import suppress
+from math import inf
+from pathlib import Path
 
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from petsc4py import PETSc
+
+GROWTH = 64 * 2**20
+"""Bytes by which a process may grow before it looks for what has no owner any more. To look takes 0.07 s, as
+long as a small solve."""
+
+_least = {"bytes": 0.0}
+"""Memory of the process after the last time it looked."""
 
 _meshes: list[Mesh] = []
 """Meshes on several ranks, whose objects the next :func:`release` frees; the same order on every rank."""
@@ -29,13 +39,25 @@ def remember(mesh: Mesh) -> None:
 
 
 def release(comm: MPI.Intracomm) -> None:
-    """Free what no longer has an owner; collective on several ranks."""
+    """Free what no longer has an owner, if there may be much of it; collective on several ranks."""
+    if comm.size == 1 and _in_use() < _least["bytes"] + GROWTH:
+        return
     gc.collect()
     if comm.size > 1:
         for own in (*(mesh.comm for mesh in _meshes), comm):
             PETSc.garbage_cleanup(own)
         _meshes.clear()
     give_back()
+    _least["bytes"] = _in_use()
+
+
+def _in_use() -> float:
+    """Bytes of this process that lie in memory; infinite where the system does not say."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+    except OSError:
+        return inf
+    return pages * resource.getpagesize()
 
 
 def give_back() -> None:
