@@ -24,6 +24,7 @@ from weakforms.results import (
     write_atomically,
 )
 from weakforms.results.io import branch_csv, dumps, require_place_for, require_writable, sole_use
+from weakforms.results.model import KINDS
 from weakforms.results.tables import csv_text, other_rows
 
 VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "1")
@@ -131,6 +132,13 @@ def test_schema_refuses(path, value):
     with pytest.raises(InputError, match=r"weakforms\.result/1") as refusal:
         validate(data)
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_schema_has_every_kind_of_point(kind):
+    data = full().to_json()
+    data["special_points"][0]["kind"] = kind
+    validate(data)
 
 
 @pytest.mark.parametrize("key", sorted(set(full().to_json()) - {"schema"}))
