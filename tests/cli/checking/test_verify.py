@@ -163,6 +163,8 @@ def test_a_log_says_what_is_planned_and_how_each_case_went(weakforms, tiny, tmp_
     assert re.search(r"(?m)2 solutions to solve, about .+ s by the times of the last run, \d+ MB$", again)
     assert sum(line.startswith("1 of 1 case: paper2.tiny passed, 1 check, ") for line in said) == 1
     assert any(line.startswith("0 of 2 solved; tube(") for line in said)  # where the work is, meanwhile
+    assert said[-1] == "drawing the report"
+    assert "] drawing the report\n" in weakforms("report", tmp_path / "out").err
 
 
 def test_a_log_tells_the_time_that_is_left_at_the_speed_of_this_run(monkeypatch):

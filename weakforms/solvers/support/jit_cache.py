@@ -170,7 +170,7 @@ def _find(name: str, forms: list[str], cache_dir: Path, timeout: int) -> tuple[l
             ready.unlink(missing_ok=True)
     try:
         ready.parent.mkdir(parents=True, exist_ok=True)
-        if _lock(ready.with_name(f"{name}.lock")) and not ready.exists():
+        if _lock(ready.with_name(f"{name}.lock")) and not ready.exists() and source.exists():
             source.unlink(missing_ok=True)  # the process that made it has ended
             for left in ready.parent.glob(f".{name}.*"):
                 shutil.rmtree(left, ignore_errors=True)

@@ -200,7 +200,6 @@ def verify(
 
     settle(None)
     solver.run(plan, progress, settle)
-    progress("drawing the report", 1, 1)
     return RunOutcome(
         profile=profile,
         selection=selection,

@@ -18,6 +18,9 @@ from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.report.report import load_run, write_report
 from weakforms.verification.report.summary import print_summary, run_status
 
+DRAWING = "drawing the report"
+"""What a log says in the meantime."""
+
 
 def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs: int, resume: bool) -> None:
     """Solve and judge cases, then write the report and print a summary.
@@ -45,13 +48,15 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
                     writes=first,
                     progress=progress,
                 )
+                if first:
+                    progress(DRAWING, 1, 1)
+                    for name in (FAULTS, RANDOM, AUDIT, COVERAGE, SCALING):
+                        keep_beside(out / name, out / "report", name)
+                    page = write_report(run, out / "report", jobs=jobs)
         except KeyboardInterrupt:
             complain("interrupted; the same command with --resume continues")
             raise typer.Exit(130) from None
         if first:
-            for name in (FAULTS, RANDOM, AUDIT, COVERAGE, SCALING):
-                keep_beside(out / name, out / "report", name)
-            page = write_report(run, out / "report", jobs=jobs)
             print_summary(run, console())
             console().print(f"report: {plain(page)}", soft_wrap=True)
     status = run_status(run)
@@ -89,11 +94,14 @@ def report(
     for name in (RANDOM, AUDIT, COVERAGE, SCALING):
         there = (folder / name, stored / name)
         keep_beside(next((path for path in there if path.is_file()), None), out or stored, name)
-    if others:
-        write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
-    written = [write_report(run, out or stored, stored=True, jobs=jobs)]
-    if as_pdf:
-        written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))
+    with progress_bar() as progress:
+        if others:
+            progress("comparing numbers with another run", 0, 1)
+            write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
+        progress(DRAWING, 0, 1)
+        written = [write_report(run, out or stored, stored=True, jobs=jobs)]
+        if as_pdf:
+            written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))
     print_summary(run, console())
     for path in written:
         console().print(f"report: {plain(path)}", soft_wrap=True)
