@@ -55,9 +55,8 @@ def manual(case: CaseOutcome) -> list[dict[str, Any]]:
             continue
         data = [s.get("parameters") or {} for s in case.solutions if s.get("problem") == name]
         used = dict.fromkeys([*(key for of in data for key in of), *_drawn(case)])
-        symbols = [
-            (declared(key) or symbol(key), key, about.scales[key]) for key in used if key in about.scales
-        ]
+        scales = about.scales
+        symbols = [(declared(key) or symbol(key), key, scales[key]) for key in used if key in scales]
         out.append(
             {
                 "about": about,
