@@ -134,10 +134,9 @@ def test_schema_refuses(path, value):
     assert "\n" not in str(refusal.value)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_schema_has_every_kind_of_point(kind):
+def test_schema_has_every_kind_of_point():
     data = full().to_json()
-    data["special_points"][0]["kind"] = kind
+    data["special_points"] = [data["special_points"][0] | {"kind": kind} for kind in KINDS]
     validate(data)
 
 
