@@ -30,8 +30,8 @@ OPENED = "energy=standard, load=gas, load_end=0.05"
 EARLY = "contact=frictionless, delta1=1.0, energy=relaxed, k=20.0, lf=6.0, p_end=5.6, s=3.0"
 ALONG = ("p", "u_max", "V", "lam1_mid", "lam2_mid", "t1_mid", "Z_front_1", "wrinkled_fraction")
 ALL_ALONG = (*ALONG, "Z_front_2", "Pi")
-LETS_GO = "phase=deflation, s=1.2, spring=unilateral"
-NO_FRICTION = "contact=frictionless, delta1=1, degree=6"
+LETS_GO = "phase=deflation, s=1.2, spring=unilateral", "phase=deflation, spring=unilateral"
+NO_FRICTION = "contact=frictionless"
 WRINKLES = "energy=relaxed, lf=6.0, u_end=3.6", "energy=relaxed, extent=full, lf=6.0, u_end=1.9"
 LOPSIDED = "energy=relaxed, extent=full, lf=6.0, secondary=True"
 UNEVEN = "extent=full, lf=6.0, secondary=True, u_end=2.1, uneven=-0.0001"
@@ -54,9 +54,10 @@ ROUND_OFF = (
     ("contact=frictionless, extent=half, s=2.2", " t2_min, uncertainty", 1e-7),
     *((EARLY, f"branch primary, {name}", 1e-7) for name in ALONG),
     (EARLY, " profile H", 1e-8),
+    ("wrinkled_tube(Af=0.4362, M=1.5, delta=3)", "(zone_closing, primary), Z", 1e-8),
     *((NO_FRICTION, f" traction_{at}, uncertainty", 2e-6) for at in ("front", "max")),
     ("phase=deflation, spring=unilateral", " kappa", 1e-6),
-    *((LETS_GO, f" traction_{at}, uncertainty", 1e-5) for at in ("front", "max")),
+    *((tube, f" traction_{at}, uncertainty", 1e-5) for tube in LETS_GO for at in ("front", "max")),
     ("kind=mirror,wrinkling, u_end=4.9", "branch wrinkling, Pi", 1e-8),
     ("kind=mirror,wrinkling, u_end=4.9", "branch wrinkling, V", 1e-8),
     *(("kind=fold,mirror,n1, low=5.0", f"branch n1, {name}", 1e-8) for name in ("Pi", "u_max", "lam1_mid")),
