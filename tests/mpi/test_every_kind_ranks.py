@@ -30,6 +30,7 @@ OPENED = "energy=standard, load=gas, load_end=0.05"
 EARLY = "contact=frictionless, delta1=1.0, energy=relaxed, k=20.0, lf=6.0, p_end=5.6, s=3.0"
 ALONG = ("p", "u_max", "V", "lam1_mid", "lam2_mid", "t1_mid", "Z_front_1", "wrinkled_fraction")
 ALL_ALONG = (*ALONG, "Z_front_2", "Pi")
+ON_LINE = "p", "delta1", "u_max", "lam1_mid", "V", "Pi"
 LETS_GO = "phase=deflation, s=1.2, spring=unilateral", "phase=deflation, spring=unilateral"
 NO_FRICTION = "contact=frictionless"
 WRINKLES = "energy=relaxed, lf=6.0, u_end=3.6", "energy=relaxed, extent=full, lf=6.0, u_end=1.9"
@@ -58,8 +59,7 @@ ROUND_OFF = (
     *((NO_FRICTION, f" traction_{at}, uncertainty", 2e-6) for at in ("front", "max")),
     ("phase=deflation, spring=unilateral", " kappa", 1e-6),
     *((tube, f" traction_{at}, uncertainty", 1e-5) for tube in LETS_GO for at in ("front", "max")),
-    ("kind=mirror,wrinkling, u_end=4.9", "branch wrinkling, Pi", 1e-8),
-    ("kind=mirror,wrinkling, u_end=4.9", "branch wrinkling, V", 1e-8),
+    *(("kind=mirror,wrinkling, u_end=4.9", f"branch wrinkling, {name}", 1e-7) for name in ON_LINE),
     *(("kind=fold,mirror,n1, low=5.0", f"branch n1, {name}", 1e-8) for name in ("Pi", "u_max", "lam1_mid")),
     ("load=gas, n=(1, 5, 15, 20)", " Lambda_n20_1", 1e-8),
     *(("n=(1, 20, 50)", f" {name}", 1e-8) for name in WAVES),
