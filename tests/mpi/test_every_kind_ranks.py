@@ -37,7 +37,7 @@ WRINKLES = "energy=relaxed, lf=6.0, u_end=3.6", "energy=relaxed, extent=full, lf
 LOPSIDED = "energy=relaxed, extent=full, lf=6.0, secondary=True"
 UNEVEN = "extent=full, lf=6.0, secondary=True, u_end=2.1, uneven=-0.0001"
 JUMP = "eigenvalue_1", "f_w"
-WAVES = ("mode_n20 meridional", "mode_n50 meridional", "mode_n50 circumferential")
+WAVES = ("mode_n20 meridional", "mode_n50 meridional", "mode_n50 circumferential", "mode_n50 normal")
 ROUND_OFF = (
     ("wrinkled_tube_threshold", " Z", 1e-8),
     *((OPENED, name, 1e-8) for name in (" Z", " Z_front_1", " wrinkled_fraction")),
@@ -55,7 +55,7 @@ ROUND_OFF = (
     ("contact=frictionless, extent=half, s=2.2", " t2_min, uncertainty", 1e-7),
     *((EARLY, f"branch primary, {name}", 1e-7) for name in ALONG),
     (EARLY, " profile H", 1e-8),
-    ("wrinkled_tube(Af=0.4362, M=1.5, delta=3)", "(zone_closing, primary), Z", 1e-8),
+    ("wrinkled_tube(Af=0.4362, M=1.5, delta=3", "(zone_closing, primary), Z", 1e-8),
     *((NO_FRICTION, f" traction_{at}, uncertainty", 2e-6) for at in ("front", "max")),
     ("phase=deflation, spring=unilateral", " kappa", 1e-6),
     *((tube, f" traction_{at}, uncertainty", 1e-5) for tube in LETS_GO for at in ("front", "max")),
