@@ -32,7 +32,10 @@ ALONG = ("p", "u_max", "V", "lam1_mid", "lam2_mid", "t1_mid", "Z_front_1", "wrin
 ALL_ALONG = (*ALONG, "Z_front_2", "Pi")
 ON_LINE = "p", "delta1", "u_max", "lam1_mid", "V", "Pi"
 LETS_GO = "phase=deflation, s=1.2, spring=unilateral", "phase=deflation, spring=unilateral"
-NO_FRICTION = "contact=frictionless"
+NO_FRICTION = tuple(
+    f"contact=frictionless, {rest}"
+    for rest in ("delta1=1, degree=6", "delta1=1.5, k=100", "delta1=2.0, lf=6.0, s=1.3")
+)
 WRINKLES = "energy=relaxed, lf=6.0, u_end=3.6", "energy=relaxed, extent=full, lf=6.0, u_end=1.9"
 LOPSIDED = "energy=relaxed, extent=full, lf=6.0, secondary=True"
 UNEVEN = "extent=full, lf=6.0, secondary=True, u_end=2.1, uneven=-0.0001"
@@ -56,7 +59,7 @@ ROUND_OFF = (
     *((EARLY, f"branch primary, {name}", 1e-7) for name in ALONG),
     (EARLY, " profile H", 1e-8),
     ("wrinkled_tube(Af=0.4362, M=1.5, delta=3", "(zone_closing, primary), Z", 1e-8),
-    *((NO_FRICTION, f" traction_{at}, uncertainty", 2e-6) for at in ("front", "max")),
+    *((tube, f" traction_{at}, uncertainty", 2e-6) for tube in NO_FRICTION for at in ("front", "max")),
     ("phase=deflation, spring=unilateral", " kappa", 1e-6),
     *((tube, f" traction_{at}, uncertainty", 1e-5) for tube in LETS_GO for at in ("front", "max")),
     *(("kind=mirror,wrinkling, u_end=4.9", f"branch wrinkling, {name}", 1e-7) for name in ON_LINE),

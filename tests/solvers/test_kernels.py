@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import ufl
 from dolfinx import fem, mesh
+from ffcx.codegeneration import integral_generator
 from mpi4py import MPI
 
 from weakforms.solvers.support import kernels
@@ -103,3 +104,15 @@ def test_code_of_another_kind_is_left_to_ffcx(tmp_path, monkeypatch):
     usual, code = assembled(form, tmp_path / "usual")
     assert "weakforms_add_product" not in code
     assert np.abs(ours - usual).max() < 1e-14 * np.abs(usual).max()
+
+
+def test_products_are_not_lost_where_no_loop_takes_them(tmp_path, monkeypatch):
+    """An ffcx that calls its treatment of loops from elsewhere gets its own loops."""
+    form = tangent("quadrilateral")
+    ours, _ = assembled(form, tmp_path / "ours")
+    generator = integral_generator.IntegralGenerator
+    usual = generator.generate_quadrature_loop.__wrapped__
+    monkeypatch.setattr(generator, "generate_quadrature_loop", usual)
+    found, code = assembled(form, tmp_path / "usual")
+    assert "weakforms_add_product" not in code
+    assert np.abs(ours - found).max() < 1e-14 * np.abs(found).max()

@@ -36,31 +36,28 @@ MARK = "-DWEAKFORMS_MULTIPLIED"
 """An argument of the C compiler without effect, which keeps modules of this generator apart in the cache."""
 
 LARGEST = 2**22
-"""Bytes of all sums of an element, which lie on the stack; where more would be needed, ffcx's loops stay."""
+"""Bytes that all sums of an element may take on the stack; where more are needed, ffcx's loops stay."""
 
 POINT = lnodes.Symbol("iq", lnodes.DataType.INT)
 """The variable of ffcx's loop over quadrature points."""
 
-UNLIKE = AssertionError, AttributeError, KeyError, NotImplementedError, TypeError, ValueError
+UNLIKE = (AssertionError, AttributeError, LookupError, NotImplementedError, TypeError, ValueError)
 """What the code of another ffcx raises, whose loops look different: they stay as they are."""
 
 Products = dict[lnodes.ArrayAccess, dict[tuple[lnodes.LExpr, ...], list[lnodes.LExpr]]]
 """For each entry of the element matrix: the other factors of its products, by their factors in the row."""
 
-_sums: list[lnodes.ArrayDecl] = []
-"""Arrays of sums for the quadrature loop whose code is being generated."""
-
-_products: list[lnodes.VariableDecl] = []
-"""Products of these arrays, which follow the loop."""
+_loops: list[tuple[list[lnodes.ArrayDecl], list[lnodes.VariableDecl]]] = []
+"""Of the quadrature loop whose code is being generated: arrays of sums, and their products, which follow the
+loop. Outside of a loop there is no place for products, and ffcx's own treatment remains."""
 
 
 def install() -> None:
     """Make ffcx write its element matrices this way, if it has such loops; repeated calls have no effect."""
-    usual = getattr(optimizer, "licm", None)
+    usual, generator = getattr(optimizer, "licm", None), integral_generator.IntegralGenerator
     if usual is not None and not getattr(usual, "multiplies", False):
-        optimizer.licm = _multiplying(usual)
-        generator = integral_generator.IntegralGenerator
         generator.generate_quadrature_loop = _with_products(generator.generate_quadrature_loop)
+        optimizer.licm = _multiplying(usual)
 
 
 def _with_products(usual: Callable) -> Callable:
@@ -68,10 +65,12 @@ def _with_products(usual: Callable) -> Callable:
 
     @functools.wraps(usual)
     def generated(*args: Any) -> list[lnodes.LNode]:
-        _sums.clear()
-        _products.clear()
-        loop = usual(*args)
-        return [*_sums, *loop, *_products]
+        _loops.append(([], []))
+        try:
+            loop = usual(*args)
+        finally:
+            sums, products = _loops.pop()
+        return [*sums, *loop, *products]
 
     return generated
 
@@ -133,23 +132,24 @@ def _multiplied(
     if across > stride or 8 * len(tables) * points * across > LARGEST:
         raise ValueError("rows overlap, or the sums need too much memory")
     starts = {own: _start(own, rows.index) for own in tables}
+    sums, added = _loops[-1]
     kept = []
     for own, start in starts.items():
-        name = lnodes.Symbol(f"sums_{rule.id()}_{len(_sums)}", lnodes.DataType.SCALAR)
+        name = lnodes.Symbol(f"sums_{rule.id()}_{len(sums)}", lnodes.DataType.SCALAR)
         parts = {
             offset: products[entry][own] for entry, (*_, offset) in places.items() if own in products[entry]
         }
         has_gaps = len(parts) * width < across
-        _sums.append(lnodes.ArrayDecl(name, (points, across), [0] if has_gaps else None))
+        sums.append(lnodes.ArrayDecl(name, (points, across), [0] if has_gaps else None))
         for offset, summed in parts.items():
             place = lnodes.ArrayAccess(name, [POINT, step * columns.index + (offset - first)])
             kept.append(lnodes.Assign(place, lnodes.Sum(summed)))
         numbers = first, stride, height, across, points
         pointers = start, lnodes.ArrayAccess(name, [0])
         element = next(iter(products)).array
-        done = lnodes.Symbol(f"added_{rule.id()}_{len(_products)}", lnodes.DataType.INT)
+        done = lnodes.Symbol(f"added_{rule.id()}_{len(added)}", lnodes.DataType.INT)
         call = lnodes.MathFunction(ADD_PRODUCT, [element, *numbers, *pointers])
-        _products.append(lnodes.VariableDecl(done, call))
+        added.append(lnodes.VariableDecl(done, call))
     return lnodes.ForRange(columns.index, columns.begin, columns.end, kept)
 
 
@@ -162,7 +162,7 @@ def _start(factors: tuple[lnodes.LExpr, ...], row: lnodes.Symbol) -> lnodes.Arra
     (table,) = factors
     permutation, entity, point, function = table.indices
     if [point.args, function.args] != [[POINT], [row]]:
-        raise ValueError("the table has not a value for each point and row")
+        raise ValueError("the table does not have a value for each point and row")
     return lnodes.ArrayAccess(table.array, [permutation, entity, 0])
 
 
